@@ -116,14 +116,14 @@ Eigen::MatrixXd MixedEffectsFit::PredictedResiduals(const Sensitivity& recording
 }
 
 Eigen::MatrixXd MixedEffectsFit::LessWeather(const Eigen::MatrixXd& errors,
-                                             const Sensitivity& recording, std::size_t day,
+                                             const Sensitivity& recording,
                                              const Eigen::LLT<Eigen::MatrixXd>& factor,
                                              double kappa) const {
   if (WeatherCount() == 0) return errors;
   const Eigen::MatrixXd white =
       Whitened(factor, recording.by_effect_parameter(Eigen::all, variations_.weather));
   const Eigen::VectorXd right = -kappa * (white.transpose() * Whitened(factor, errors.reshaped()));
-  Eigen::MatrixXd information = gram_.block(OwnOf(day), OwnOf(day), WeatherCount(), WeatherCount());
+  Eigen::MatrixXd information = kappa * Gram(white);
   information.diagonal() += weather_sd_.cwiseAbs2().cwiseInverse();
   return errors + ErrorsBy(information.llt().solve(right), recording);
 }

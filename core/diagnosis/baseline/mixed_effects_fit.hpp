@@ -46,10 +46,9 @@ class MixedEffectsFit {
   /// The errors of a day after the whole change, if they were linear.
   Eigen::MatrixXd PredictedResiduals(const Sensitivity& recording, std::size_t day) const;
 
-  /// What the most probable weather of a day leaves of these errors of a boat.
+  /// What the most probable weather of a recording leaves of these errors of a boat.
   Eigen::MatrixXd LessWeather(const Eigen::MatrixXd& errors, const Sensitivity& recording,
-                              std::size_t day, const Eigen::LLT<Eigen::MatrixXd>& factor,
-                              double kappa) const;
+                              const Eigen::LLT<Eigen::MatrixXd>& factor, double kappa) const;
 
   const Eigen::VectorXd& Coefficients() const { return coefficients_; }
   Eigen::VectorXd FixedEffects() const;

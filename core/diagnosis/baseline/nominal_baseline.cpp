@@ -277,7 +277,7 @@ class BaselineEstimation {
                                            const MixedEffectsFit& fit) const {
     std::vector<Eigen::MatrixXd> left;
     for (std::size_t day = 0; day < errors.size(); ++day) {
-      left.push_back(fit.LessWeather(errors[day], sensitivities_[day], day, factor_, kappa_));
+      left.push_back(fit.LessWeather(errors[day], sensitivities_[day], factor_, kappa_));
     }
     return left;
   }

@@ -94,7 +94,7 @@ TEST_F(MixedEffectsFitTest, TakesTheWeatherOfABoatAway) {
     const Sensitivity& recording = recordings_[day];
     const Eigen::MatrixXd errors =
         noise_[day] - Reshaped(weather_[day] * recording.by_effect_parameter.col(Weather()));
-    EXPECT_LT((fit_.LessWeather(errors, recording, day, factor_, 1.0) - noise_[day]).norm(),
+    EXPECT_LT((fit_.LessWeather(errors, recording, factor_, 1.0) - noise_[day]).norm(),
               0.5 * noise_[day].norm());
   }
 }
