@@ -19,7 +19,7 @@ constexpr double kWantedPower = kDiagnosis.testability.power;
 constexpr int kNodes = 15;
 // The distance that an effect moves errors grows with the square of its size as long as it acts
 // linearly, so that few steps do.
-constexpr int kSizeSteps = 5;
+constexpr int kSizeSteps = 8;
 constexpr double kSizeTolerance = 0.01;
 constexpr double kTolerance = 1e-3;        // of a square
 constexpr double kBeyondAnyEffect = 1e12;  // of a square, over what a nominal boat leaves
@@ -61,7 +61,7 @@ class DaysAhead {
     double power = 0.0;
     for (const Day& day : days_) {
       const bool is_beyond =
-          !squared_limit_ || day.squared_gap + shift.squared_gap > *squared_limit_;
+          !squared_limit_ || day.squared_gap + shift.AddedToSquaredGap() > *squared_limit_;
       const double least = is_beyond ? day.material : day.named;
       power += least <= 0.0 ? 1.0 : NoncentralTail(shift.noncentrality / day.noise, least);
     }
@@ -135,14 +135,11 @@ class DaysAhead {
   std::vector<Day> days_;
 };
 
-/// By how much an effect has to move the errors further, in square, for PowerOf to reach
-/// kWantedPower.
-double FactorFor(const ErrorShift& shift, const CandidateEffect& candidate,
-                 const PresentWeather& weather, const DayToDay& days) {
+/// How many times as large an effect has to be for PowerOf to reach kWantedPower.
+double SizeRatioFor(const ErrorShift& shift, const CandidateEffect& candidate,
+                    const PresentWeather& weather, const DayToDay& days) {
   const DaysAhead ahead(candidate, weather, days);
-  const auto power = [&](double factor) {
-    return ahead.PowerOf({factor * shift.noncentrality, factor * shift.squared_gap});
-  };
+  const auto power = [&](double square) { return ahead.PowerOf(shift.Times(std::sqrt(square))); };
   double low = 0.0;
   double high = 1.0;
   while (power(high) < kWantedPower && high < kBeyondAnyEffect) {
@@ -153,42 +150,61 @@ double FactorFor(const ErrorShift& shift, const CandidateEffect& candidate,
     const double middle = 0.5 * (low + high);
     (power(middle) < kWantedPower ? low : high) = middle;
   }
-  return high;
+  return std::sqrt(high);
 }
 
 /// How one parameter of an effect moves the errors of the nominal boat.
 class ParameterShift {
  public:
   ParameterShift(const Effect& effect, std::size_t parameter, const DiagnosisProblem& problem,
-                 const Eigen::VectorXd& scale)
+                 const Eigen::VectorXd& scale, std::optional<double> squared_limit)
       : effect_(effect),
         parameter_(parameter),
         metric_(problem.metric),
         scale_(scale),
         error_model_(ErrorModelOf(problem.runs, problem.nominal.boat)),
-        nominal_(error_model_({})),
-        white_nominal_(metric_.Whiten(nominal_)) {}
+        own_(error_model_({})),
+        own_squared_gap_(SquaredGap(own_)),
+        is_nominal_(own_squared_gap_ <= squared_limit.value_or(0.0)) {}
 
   /// How far the parameter at `value` moves the errors.
   ErrorShift At(double value) const {
+    const Eigen::MatrixXd shift = ShiftBy(value);
+    const double alone = SquaredGap(shift);
+    // What an unknown cause does to a recording is no error of a nominal day.
+    const double with_own = is_nominal_ ? SquaredGap(own_ + shift) - own_squared_gap_ - alone : 0.0;
+    return {metric_.SquaredMahalanobis(metric_.Whiten(shift)), alone, with_own};
+  }
+
+ private:
+  // A boat with the effect errs by what its model would take off. Large turns of a compass are far
+  // from linear; a model of one that is turned the other way errs as the nominal one does on them.
+  Eigen::MatrixXd ShiftBy(double value) const {
+    if (effect_.Facts().hook == Hook::kHeading) return ErrorsOfModelWith(-value) - own_;
+    return own_ - ErrorsOfModelWith(value);
+  }
+
+  Eigen::MatrixXd ErrorsOfModelWith(double value) const {
     ModelledEffect modelled{&effect_, {}};
     for (const EffectParameter& other : effect_.Parameters()) {
       modelled.values.push_back(other.prior_mean);
     }
     modelled.values[parameter_] = value;
-    const Eigen::MatrixXd errors = error_model_({modelled});
-    return {metric_.SquaredMahalanobis(metric_.Whiten(errors) - white_nominal_),
-            SquaredGaps(errors - nominal_, scale_, kAllChannels).mean()};
+    return error_model_({modelled});
   }
 
- private:
+  double SquaredGap(const Eigen::MatrixXd& errors) const {
+    return SquaredGaps(errors, scale_, kAllChannels).mean();
+  }
+
   const Effect& effect_;
   std::size_t parameter_;
   const ResidualMetric& metric_;
   const Eigen::VectorXd& scale_;
   ErrorModel error_model_;
-  Eigen::MatrixXd nominal_;
-  Eigen::VectorXd white_nominal_;
+  Eigen::MatrixXd own_;  ///< errors of the nominal boat on the recording
+  double own_squared_gap_ = 0.0;
+  bool is_nominal_ = false;  ///< a nominal day may leave as much
 };
 
 /// What decides whether an effect shows, besides what it does to the errors.
@@ -226,25 +242,35 @@ CandidateEffect CandidateOf(const Effect& effect, const PresentWeather& weather)
 /// The smallest size between zero and `end`; nothing where not even the end of the range shows.
 std::optional<double> DetectableTowards(double end, const ParameterShift& shift,
                                         const EffectParameter& parameter, const Gate& gate) {
-  double size = std::min(parameter.typical, std::abs(end));
+  const double largest = std::abs(end);
+  double hidden = 0.0;          // the largest size that is known not to show
+  std::optional<double> shown;  // the smallest one that is known to
+  double size = std::min(parameter.typical, largest);
   for (int step = 0; step < kSizeSteps; ++step) {
     const ErrorShift moved = shift.At(std::copysign(size, end));
     if (moved.noncentrality <= 0.0) return std::nullopt;
     CandidateEffect candidate = gate.candidate;
     candidate.traits.score += CostOf(size / parameter.typical, moved.noncentrality, gate);
-    const double ratio = std::sqrt(FactorFor(moved, candidate, gate.weather, gate.days));
+    const double ratio = SizeRatioFor(moved, candidate, gate.weather, gate.days);
     if (std::abs(ratio - 1.0) < kSizeTolerance) return size;
-    if (size >= std::abs(end) && ratio > 1.0) return std::nullopt;
-    size = std::min(size * ratio, std::abs(end));
+    if (ratio > 1.0) {
+      hidden = size;
+    } else {
+      shown = size;
+    }
+    if (hidden >= largest) return std::nullopt;
+    size = std::min(size * ratio, largest);
+    const bool is_known = size <= hidden || (shown && size >= *shown);
+    if (is_known) size = 0.5 * (hidden + shown.value_or(largest));
   }
-  return size < std::abs(end) ? std::optional(size) : std::nullopt;
+  return size < largest ? std::optional(size) : std::nullopt;
 }
 
 DetectableSize DetectableSizeOf(const Effect& effect, std::size_t place,
                                 const DiagnosisProblem& problem, const Eigen::VectorXd& scale,
                                 const Gate& gate) {
   const EffectParameter& parameter = effect.Parameters()[place];
-  const ParameterShift shift(effect, place, problem, scale);
+  const ParameterShift shift(effect, place, problem, scale, gate.days.squared_limit);
   DetectableSize detectable{std::string(parameter.name), std::nullopt, std::string(parameter.unit)};
   std::optional<double> largest = 0.0;
   for (const double end : {parameter.lower, parameter.upper}) {
@@ -297,6 +323,10 @@ DayToDay DayToDayOf(const NominalBaseline& nominal, const std::vector<LeftOutDay
   days.squared_gap = OneMoreDayOf(log_gaps, kDiagnosis.gap.minimum_sd);
   days.squared_limit = SquaredLimitOfDays(squared_gaps);
   return days;
+}
+
+ErrorShift ErrorShift::Times(double size) const {
+  return {size * size * noncentrality, size * size * squared_gap, size * with_own};
 }
 
 double PowerOf(const ErrorShift& shift, const CandidateEffect& candidate,

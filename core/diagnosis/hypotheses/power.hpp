@@ -40,7 +40,12 @@ DayToDay DayToDayOf(const NominalBaseline& nominal, const std::vector<LeftOutDay
 /// How far an effect moves the errors.
 struct ErrorShift {
   double noncentrality = 0.0;  ///< squared Mahalanobis distance, by the metric
-  double squared_gap = 0.0;    ///< added to G^2
+  double squared_gap = 0.0;    ///< G^2 of the shift alone
+  double with_own = 0.0;       ///< twice the product of the shift and the recording's own errors
+
+  double AddedToSquaredGap() const { return squared_gap + with_own; }
+  /// Of an effect so many times as large that acts linearly.
+  ErrorShift Times(double size) const;
 };
 
 /// An effect, beside the weather that is there, before it explains anything.

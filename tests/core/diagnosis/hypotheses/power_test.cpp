@@ -83,8 +83,8 @@ class PowerTest : public ::testing::Test {
     for (int trial = 0; trial < kTrials; ++trial) {
       const double t = student(engine);
       const double noise = std::exp(days.noise.log_mean + days.noise.log_sd * t);
-      const double squared_gap =
-          std::exp(days.squared_gap.log_mean + days.squared_gap.log_sd * t) + shift.squared_gap;
+      const double squared_gap = std::exp(days.squared_gap.log_mean + days.squared_gap.log_sd * t) +
+                                 shift.AddedToSquaredGap();
       Eigen::VectorXd errors(static_cast<Eigen::Index>(metric_.ExpectedSquare()));
       for (double& error : errors) error = std::sqrt(noise) * normal(engine);
       errors[0] += std::sqrt(shift.noncentrality);
@@ -97,14 +97,13 @@ class PowerTest : public ::testing::Test {
   ErrorShift Detectable(const ErrorShift& direction, double cost) const {
     double low = 0.0;
     double high = 1e6;
-    const auto at = [&](double factor) {
-      return ErrorShift{factor * direction.noncentrality, factor * direction.squared_gap};
-    };
     for (int i = 0; i < 60; ++i) {
       const double middle = 0.5 * (low + high);
-      (PowerOf(at(middle), {{.score = cost}}, calm_, Days()) < kPower ? low : high) = middle;
+      const double power =
+          PowerOf(direction.Times(std::sqrt(middle)), {{.score = cost}}, calm_, Days());
+      (power < kPower ? low : high) = middle;
     }
-    return at(high);
+    return direction.Times(std::sqrt(high));
   }
 
   // The nodes over the days leave half a node of a fifteenth, besides the draws' own scatter.
@@ -144,9 +143,11 @@ TEST_F(PowerTest, IsTheShareOfRecordingsThatAreCalled) {
 TEST_F(PowerTest, AnEffectOfTheDetectableSizeIsCalledInNineOfTenAmongDifferentDays) {
   left_out_ = {{1.7, 1.5}, {0.7, 0.9}, {0.8, 1.1}, {1.4, 1.9}};
   const double expected = metric_.ExpectedSquare();
-  // Effects that move the weighted errors, the size of the gap, and both.
+  // Effects that move the weighted errors, the size of the gap, and both; and with the recording's
+  // own errors or against them.
   for (const ErrorShift& direction :
-       {ErrorShift{expected, 0.01}, ErrorShift{0.1 * expected, 1.0}, ErrorShift{expected, 1.0}}) {
+       {ErrorShift{expected, 0.01}, ErrorShift{0.1 * expected, 1.0}, ErrorShift{expected, 1.0},
+        ErrorShift{0.1 * expected, 1.0, 0.5}, ErrorShift{0.1 * expected, 1.0, -0.5}}) {
     const ErrorShift shift = Detectable(direction, 6.0);
     EXPECT_NEAR(ShareCalled(shift, 6.0), kPower, kTolerance)
         << "noncentrality " << shift.noncentrality << ", gap " << shift.squared_gap;
@@ -158,6 +159,15 @@ TEST_F(PowerTest, DaysThatErrMoreWhereTheyTakeNoPartAskForLargerEffects) {
   const double within = Detectable(direction, 6.0).noncentrality;
   left_out_ = {{1.7, 1.5}, {0.7, 0.9}, {0.8, 1.1}, {1.4, 1.9}};
   EXPECT_GT(Detectable(direction, 6.0).noncentrality, within);
+}
+
+// Where too much is left for a cause to be named, an effect shows by the gap alone.
+TEST_F(PowerTest, AnEffectAgainstTheRecordingsOwnErrorsHasToBeLarger) {
+  left_out_ = {{8.0, 1.5}, {8.1, 0.9}, {7.9, 1.1}, {8.0, 1.9}};
+  const double alone = Detectable({metric_.ExpectedSquare(), 1.0, 0.0}, 6.0).squared_gap;
+  const ErrorShift against = Detectable({metric_.ExpectedSquare(), 1.0, -0.5}, 6.0);
+  EXPECT_NEAR(against.AddedToSquaredGap(), alone, 1e-6 * alone);
+  EXPECT_GT(against.squared_gap, alone);
 }
 
 TEST_F(PowerTest, NothingIsCalledAsOftenAsTheLimitLeaves) {
@@ -283,6 +293,11 @@ class GateTest : public ::testing::Test {
     });
   }
 
+  double SquaredGapOf(const PreparedDataset& recording, const Eigen::VectorXd& scale) const {
+    const FreeRuns runs(recording, model_.model, kDiagnosis.horizons.main_s);
+    return SquaredGaps(runs.Errors(nominal_->boat), scale, kAllChannels).mean();
+  }
+
   static constexpr double kNominalGain = 1.0;
   const Effect* effect_ = FindEffect("thruster_imbalance");
   const std::vector<const Effect*> library_ = {effect_};
@@ -308,6 +323,33 @@ TEST_F(GateTest, AnEffectOfTheDetectableSizeShowsAsOftenAsStated) {
     shown += Shows(SameManoeuvres({{effect_, {sign * *sizes[0].size}}}, 1000 + trial)) ? 1.0 : 0.0;
   }
   EXPECT_THAT(shown, IsBinomial(kTrials, kPower)) << "at a size of " << *sizes[0].size;
+}
+
+// A compass that is turned against its error of the day makes less of a gap. Days leave too much
+// for a cause to be named, so that the gap alone decides: that of nine days of ten.
+TEST_F(GateTest, AnEffectOfTheDetectableSizeMakesItsGapOnThisRecordingInEitherSense) {
+  const Effect* compass = FindEffect("heading_bias");
+  constexpr double kErrorOfTheDay = 0.01;
+  constexpr std::uint64_t kNoise = 100;
+  const DayToDay days =
+      DayToDayOf(*nominal_, {{80.0, 20.0}, {81.0, 22.0}, {79.0, 18.0}, {80.0, 25.0}});
+  const Eigen::VectorXd scale = NoiseFloorOf(reference_runs_, nominal_->boat).scale;
+  const PreparedDataset recording = SameManoeuvres({{compass, {kErrorOfTheDay}}}, kNoise);
+  const double own = SquaredGapOf(recording, scale);
+  ASSERT_LT(own, *days.squared_limit);
+  const auto sizes = Of(recording, [&](const DiagnosisProblem& problem) {
+    return DetectableSizesOf(*compass, problem, {problem.metric}, scale, days, kNominalGain);
+  });
+  ASSERT_EQ(sizes.size(), 1U);
+  ASSERT_TRUE(sizes[0].size.has_value());
+  const auto added = [&](double turn) {
+    return SquaredGapOf(SameManoeuvres({{compass, {kErrorOfTheDay + turn}}}, kNoise), scale) - own;
+  };
+  const double with = added(*sizes[0].size);
+  const double against = added(-*sizes[0].size);
+  EXPECT_GT(with, 1.2 * against) << "otherwise the day's own error hardly counts";
+  // The size is told to 1 %, its square to 2; the tenth of fifteen days stands for a tenth.
+  EXPECT_NEAR(against, *days.squared_limit - days.squared_gap.Quantile(0.1), 0.05 * against);
 }
 
 }  // namespace
