@@ -21,10 +21,10 @@ void AddStructureOptions(CLI::App& command, IdentifyChoices& choices) {
   command
       .add_option(
           "--structure", choices.structure,
-          "of the model: fossen, the physical form, with delays between the channels; static, the "
-          "paper's free coefficients, whose thrust follows the command at once; dynamic, the same "
-          "with a first-order lag; auto (default): fossen, or static where it predicts data set "
-          "aside well, and with options that only it has")
+          "of the model: fossen (default), the physical form, with delays between the channels; "
+          "static, the paper's free coefficients, whose thrust follows the command at once, which "
+          "options that only they have choose by themselves; dynamic, the same with a first-order "
+          "lag; auto: fossen, or static where it predicts data set aside well")
       ->type_name("NAME")
       ->check(CLI::IsMember(StructureNames()).description(""));
   command

@@ -21,6 +21,11 @@ constexpr std::uint32_t kReplicatesPerTimeout = 10;
 IdentifyRequest RequestOf(const std::string& vehicle_id, const IdentifyArguments& arguments) {
   const IdentifyChoices& choices = arguments.choices;
   const IdentifyOptions options = choices.Options(1);
+  if (choices.structure == "auto") {
+    throw UsageError(
+        "--structure auto belongs to --log: with --vehicle-id the daemon's configuration lets the "
+        "data choose, identification { structure: \"auto\" }; leave it out");
+  }
   if (choices.sampling_period_s || choices.interval_level || choices.threads ||
       choices.parametric_replicates) {
     throw UsageError(
@@ -30,9 +35,7 @@ IdentifyRequest RequestOf(const std::string& vehicle_id, const IdentifyArguments
   IdentifyRequest request;
   request.correlation_id = NewCorrelationId();
   request.vehicle_id = vehicle_id;
-  if (choices.structure && choices.structure != "auto") {
-    request.structure = options.regression.structure;
-  }
+  if (choices.structure) request.structure = options.regression.structure;
   if (choices.ChooseDeadZone()) {
     request.dead_zone_source = options.dead_zone_source;
     request.dead_zone = options.regression.dead_zone;

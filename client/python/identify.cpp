@@ -26,7 +26,7 @@ void ChooseDeadZone(const DeadZoneArgument& argument, IdentifyChoices& choices) 
 
 ScoredIdentification Identified(
     const OneOrMore& recordings, const std::optional<VehicleOrFile>& vehicle,
-    const std::string& structure, const std::optional<std::string>& parameterization,
+    const std::optional<std::string>& structure, const std::optional<std::string>& parameterization,
     const std::optional<DeadZoneArgument>& dead_zone, const std::optional<std::string>& estimator,
     const std::optional<std::string>& preset, std::optional<double> sampling_period,
     std::optional<std::size_t> replicates, std::optional<std::uint32_t> bootstrap,
@@ -68,7 +68,7 @@ ScoredIdentification Identified(
 void AddIdentify(py::module_& module) {
   module.def(
       "identify", &Identified, py::arg("recordings"), py::arg("vehicle") = py::none(),
-      py::arg("structure") = "auto", py::kw_only(), py::arg("parameterization") = py::none(),
+      py::arg("structure") = py::none(), py::kw_only(), py::arg("parameterization") = py::none(),
       py::arg("dead_zone") = py::none(), py::arg("estimator") = py::none(),
       py::arg("preset") = py::none(), py::arg("sampling_period") = py::none(),
       py::arg("replicates") = py::none(), py::arg("bootstrap") = py::none(),
@@ -83,7 +83,8 @@ void AddIdentify(py::module_& module) {
       "Args:\n"
       "    recordings: a Recording, or several of one boat.\n"
       "    vehicle: a Vehicle or the path of a vehicle file, in place of the recordings' own.\n"
-      "    structure: 'fossen', 'static', 'dynamic', or 'auto' for what predicts better.\n"
+      "    structure: 'fossen' (default), 'static' (with options that only it has), 'dynamic', or\n"
+      "        'auto' for what predicts better.\n"
       "    parameterization: of the propellers, 'propeller' or 'paper'.\n"
       "    dead_zone: two limits in shares of full command, or 'identify'.\n"
       "    estimator: 'auto', 'weak-iv', 'output-error' or 'one-step'.\n"

@@ -56,7 +56,7 @@ std::string WithOptionNames(const Refusal& refusal) {
 }  // namespace
 
 const OptionNames& StructureNames() {
-  static const OptionNames names = {"auto", "static", "dynamic", "fossen"};
+  static const OptionNames names = {"fossen", "static", "dynamic", "auto"};
   return names;
 }
 
@@ -121,7 +121,19 @@ std::optional<std::string_view> IdentifyChoices::OptionOfFreeCoefficients() cons
 }
 
 bool IdentifyChoices::LeaveStructureToData() const {
-  return structure.value_or("auto") == "auto" && !OptionOfFreeCoefficients();
+  return structure == "auto" && !OptionOfFreeCoefficients();
+}
+
+Structure IdentifyChoices::ChosenStructure() const {
+  const auto option = OptionOfFreeCoefficients();
+  if (structure == "fossen" && option) {
+    throw UsageError(std::string(*option) +
+                     " belongs to --structure static and dynamic: fossen has one estimator, which "
+                     "works on the readings as they are, and one set of parameters");
+  }
+  if (structure == "dynamic") return Structure::kFirstOrderDynamic;
+  return structure.value_or("fossen") == "fossen" && !option ? Structure::kFossen
+                                                             : Structure::kStaticQuadratic;
 }
 
 std::optional<Estimator> IdentifyChoices::ChosenEstimator() const {
@@ -156,16 +168,7 @@ IdentifyOptions IdentifyChoices::Options(std::size_t recordings) const {
   if (preset) options.prepare = PrepareOptionsOf(PresetNamed(*preset));
   if (sampling_period_s) options.prepare.sampling_period_s = sampling_period_s;
   if (parameterization == "paper") options.regression.parameterization = Parameterization::kPaper;
-  if (structure == "fossen") {
-    if (const auto option = OptionOfFreeCoefficients()) {
-      throw UsageError(
-          std::string(*option) +
-          " belongs to --structure static and dynamic: fossen has one estimator, which "
-          "works on the readings as they are, and one set of parameters");
-    }
-    options.regression.structure = Structure::kFossen;
-  }
-  if (structure == "dynamic") options.regression.structure = Structure::kFirstOrderDynamic;
+  options.regression.structure = ChosenStructure();
   options.regression.include_reverse = include_rr;
   options.regression.recording_bias = ChosenRecordingBias(recordings);
   if (identify_dead_zone) options.dead_zone_source = DeadZoneSource::kIdentified;

@@ -14,7 +14,7 @@ namespace telltale {
 /// How to identify, in the words of a user. What is left unset takes the default of whoever
 /// identifies. The options of the command line are called as the comments say.
 struct IdentifyChoices {
-  std::optional<std::string> structure;         ///< StructureNames()
+  std::optional<std::string> structure;         ///< StructureNames(); see ChosenStructure()
   std::optional<std::string> parameterization;  ///< ParameterizationNames()
   std::optional<DeadZone> dead_zone;            ///< shares of full command
   bool identify_dead_zone = false;              ///< in place of dead_zone: by the data
@@ -36,7 +36,7 @@ struct IdentifyChoices {
   /// what this version cannot do, or a value out of its range.
   IdentifyOptions Options(std::size_t recordings) const;
 
-  /// Whether the data are to choose the structure: none is named, nor an option of one alone.
+  /// Whether the data are to choose the structure: auto is named, and no option of one alone.
   bool LeaveStructureToData() const;
 
   bool ChooseDeadZone() const { return dead_zone || identify_dead_zone; }
@@ -48,6 +48,10 @@ struct IdentifyChoices {
 
   /// The first option given that the physical form has no use for.
   std::optional<std::string_view> OptionOfFreeCoefficients() const;
+
+  /// The one named, else free coefficients where an option of theirs is given, else the physical
+  /// form. Throws: UsageError where the physical form is named beside such an option.
+  Structure ChosenStructure() const;
 
   RecordingBiasModel ChosenRecordingBias(std::size_t recordings) const;
 

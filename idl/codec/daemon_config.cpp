@@ -61,12 +61,12 @@ IntakeLimits ReadIntake(FieldReader reader) {
 }
 
 std::optional<Structure> ReadStructure(FieldReader& reader) {
-  const std::string name = reader.Text("structure", "auto");
+  const std::string name = reader.Text("structure", "fossen");
   if (name == "static") return Structure::kStaticQuadratic;
   if (name == "dynamic") return Structure::kFirstOrderDynamic;
   if (name == "fossen") return Structure::kFossen;
   if (name != "auto") {
-    reader.Fail("structure", '"' + name + '"', "one of static, dynamic, fossen, auto");
+    reader.Fail("structure", '"' + name + '"', "one of fossen, static, dynamic, auto");
   }
   return std::nullopt;
 }

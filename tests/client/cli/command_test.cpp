@@ -193,8 +193,9 @@ TEST_F(CommandTest, OptionsOfThePaperDoNotGoWithThePhysicalForm) {
 
 /// The twin's sensors are all that keeps it and its model apart.
 TEST_F(CommandTest, IdentifySaysWhichEstimatorTheDataChoseAndWhy) {
-  const CommandOutcome outcome = Telltale({"identify", "--log", Path("log"), "--vehicle",
-                                           Path("boat.textproto"), "--out", Path("model.json")});
+  const CommandOutcome outcome =
+      Telltale({"identify", "--log", Path("log"), "--vehicle", Path("boat.textproto"),
+                "--structure", "static", "--out", Path("model.json")});
   EXPECT_EQ(outcome.exit_code, kExitSuccess) << outcome.err;
   EXPECT_THAT(outcome.out, AllOf(HasSubstr(", estimated by output error, h ="),
                                  HasSubstr("Estimator chosen: output error, since")));
@@ -216,8 +217,15 @@ TEST_F(CommandTest, IdentifySaysWhichStructureTheDataChoseAndWhy) {
   ASSERT_TRUE(model) << model.error().Message();
   EXPECT_EQ(model->structure, Structure::kStaticQuadratic);
   EXPECT_THAT(model->provenance.structure_choice, HasSubstr("of constant velocity"));
-  // An option that only free coefficients have names them.
-  EXPECT_THAT(Identify({}).out, Not(HasSubstr("Structure chosen")));
+}
+
+TEST_F(CommandTest, AnOptionThatOnlyFreeCoefficientsHaveNamesThem) {
+  for (const std::vector<std::string>& structure :
+       std::vector<std::vector<std::string>>{{}, {"--structure", "auto"}}) {
+    const CommandOutcome outcome = Identify(structure);
+    EXPECT_EQ(outcome.exit_code, kExitSuccess) << outcome.err;
+    EXPECT_THAT(outcome.out, AllOf(HasSubstr("W11af"), Not(HasSubstr("Structure chosen"))));
+  }
 }
 
 TEST_F(CommandTest, IdentifyUsesTheEstimatorThatIsNamed) {
@@ -293,10 +301,9 @@ TEST_F(CommandTest, AModelOfOneSecondIsScoredOverTheHorizonsThatItHas) {
 }
 
 /// A boat whose propellers always turn alike shows reverse thrust in RR alone.
-TEST_F(CommandTest, AModelOfThePhysicalFormIsIdentifiedValidatedAndCompared) {
-  const CommandOutcome outcome =
-      Telltale({"identify", "--log", Path("log"), "--vehicle", Path("boat.textproto"),
-                "--structure", "fossen", "--out", Path("model.json")});
+TEST_F(CommandTest, TheDefaultIsThePhysicalFormWhichIsValidatedAndCompared) {
+  const CommandOutcome outcome = Telltale({"identify", "--log", Path("log"), "--vehicle",
+                                           Path("boat.textproto"), "--out", Path("model.json")});
   EXPECT_EQ(outcome.exit_code, kExitSuccess) << outcome.err;
   EXPECT_THAT(outcome.out,
               AllOf(HasSubstr("Parameters of the physical form"), HasSubstr("delay_commands"),

@@ -35,7 +35,7 @@ TEST(DaemonConfig, AnEmptyFileMeansTheDefaultsOfTheSchema) {
   EXPECT_EQ(config->identification.bootstrap_replicates, 1000u);
   EXPECT_EQ(config->identification.interval_level, 0.95);
   EXPECT_EQ(config->identification.queue_limit, 1024u);
-  EXPECT_EQ(config->identification.structure, std::nullopt);
+  EXPECT_EQ(config->identification.structure, Structure::kFossen);
   EXPECT_EQ(config->quality_period_s, 1.0);
   EXPECT_EQ(config->log_level, "info");
   EXPECT_FALSE(config->http);
@@ -246,7 +246,7 @@ INSTANTIATE_TEST_SUITE_P(
         ConfigFault{"identification { interval_level: 1 }", "identification.interval_level", "1",
                     "[0.5, 0.999]"},
         ConfigFault{"identification { structure: \"best\" }", "identification.structure",
-                    "\"best\"", "one of static, dynamic, fossen, auto"},
+                    "\"best\"", "one of fossen, static, dynamic, auto"},
         ConfigFault{"identification { queue_limit: 0 }", "identification.queue_limit", "0",
                     "[1, 10000]"},
         ConfigFault{"http { port: 65536 }", "http.port", "65536", "[0, 65535]"},

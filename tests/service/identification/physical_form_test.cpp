@@ -14,13 +14,14 @@ using ::testing::HasSubstr;
 
 using LivePhysicalForm = ServiceTest;
 
-TEST_F(LivePhysicalForm, IsIdentifiedPublishedAndKept) {
+TEST_F(LivePhysicalForm, IsTheDefaultIdentifiedPublishedAndKept) {
+  ConfigureIdentification("");
   const auto file = folder_.Path() / "model.json";
   {
     const auto daemon = StartDaemon();
     Replay(SimulatedRecording(testing::StableBoat(), 0.0, 90.0, 4));
-    const auto identify = Start({"identify", "--vehicle-id", kVehicleId, "--structure", "fossen",
-                                 "--out", file, "--timeout", "500"});
+    const auto identify =
+        Start({"identify", "--vehicle-id", kVehicleId, "--out", file, "--timeout", "500"});
     ASSERT_EQ(identify->Wait(), 0) << identify->output();
     const auto model = ParseModelJson(*ReadFile(file));
     ASSERT_TRUE(model) << model.error().Message();
@@ -34,14 +35,20 @@ TEST_F(LivePhysicalForm, IsIdentifiedPublishedAndKept) {
   EXPECT_THAT(watch->output(), AllOf(HasSubstr("\"FOSSEN\""), HasSubstr("\"Xuu\"")));
 }
 
-TEST_F(LivePhysicalForm, IsChosenByTheDataUnlessTheConfigurationNamesAStructure) {
-  ConfigureIdentification("");
+TEST_F(LivePhysicalForm, IsChosenByTheDataWhereTheConfigurationSaysSo) {
+  ConfigureIdentification("structure: \"auto\"");
   const auto daemon = StartDaemon();
   Replay(SimulatedRecording(testing::StableBoat(), 0.0, 90.0, 4));
   const auto identify = Start({"identify", "--vehicle-id", kVehicleId, "--timeout", "500"});
   ASSERT_EQ(identify->Wait(), 0) << identify->output();
   // A minute and a half holds fewer than the ten free runs that free coefficients need.
   EXPECT_THAT(identify->output(), HasSubstr("Structure chosen: physical form"));
+}
+
+TEST_F(LivePhysicalForm, LeavesAChoiceByTheDataToTheConfiguration) {
+  const auto identify = Start({"identify", "--vehicle-id", kVehicleId, "--structure", "auto"});
+  EXPECT_EQ(identify->Wait(), 2);
+  EXPECT_THAT(identify->output(), HasSubstr("the daemon's configuration"));
 }
 
 TEST_F(LivePhysicalForm, TakesNoOptionOfFreeCoefficients) {
