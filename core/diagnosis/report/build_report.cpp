@@ -10,6 +10,7 @@
 #include "telltale/core/base/version.hpp"
 #include "telltale/core/diagnosis/delays/delay_difference.hpp"
 #include "telltale/core/diagnosis/diagnosis_constants.hpp"
+#include "telltale/core/diagnosis/hypotheses/detectable_size.hpp"
 #include "telltale/core/diagnosis/hypotheses/onset.hpp"
 #include "telltale/core/diagnosis/hypotheses/present_weather.hpp"
 #include "telltale/core/diagnosis/hypotheses/testability.hpp"
