@@ -10,42 +10,10 @@
 #include "telltale/core/effects/augmented_model.hpp"
 #include "telltale/core/identification/identification.hpp"
 #include "telltale/core/identification/physical_model.hpp"
-#include "telltale/core/vessel/motion.hpp"
+#include "telltale/core/validation/scores.hpp"
 #include "telltale/core/vessel/vessel_model.hpp"
 
 namespace telltale {
-
-/// One-step score of one velocity: the paper's R2 and MAE, and the R2 of predicting no change. An
-/// R2 is NaN when the measured velocity never changes.
-struct OneStepScore {
-  double r2 = 0.0;
-  double mae = 0.0;  ///< m/s or rad/s
-  double constant_velocity_r2 = 0.0;
-};
-
-/// Free-run score of one velocity over one horizon, over all instants after the first of every run.
-/// A model that diverges within a run has infinite errors. The noise floor is
-/// PreparedDataset::nu_noise, the uncertainty of the measured velocities: errors against them are
-/// no smaller. It is a lower bound: noise slower than white, the uncertain start of a run and the
-/// smoothing of true transients add to it.
-struct FreeRunScore {
-  double rmse = 0.0;  ///< m/s or rad/s
-  double mae = 0.0;
-  double r2 = 0.0;
-  double constant_velocity_rmse = 0.0;  ///< holding the initial velocity
-  double noise_floor = 0.0;             ///< one sigma of the measured velocity
-};
-
-struct FreeRunScores {
-  double horizon_s = 0.0;
-  std::array<FreeRunScore, 3> velocity;  ///< surge, sway, yaw
-  double position_rmse_m = 0.0;          ///< at the end of the horizon
-  std::size_t windows = 0;
-};
-
-/// Whether a model diverges in these free runs: an error reaches `limits`, m/s and rad/s, or is
-/// no number.
-bool Diverges(const FreeRunScores& scores, const Nu& limits);
 
 inline constexpr double kLongestHorizonS = 600.0;
 
