@@ -50,6 +50,16 @@ run --set development --cases 4 --jobs 2 -- --seed 7
 grep -q -- '--seed 7$' "$sandbox/calls" || fail "options after -- do not reach telltale diagnose"
 grep -q '^| 4 cases | reports |' "$sandbox/said" || fail "it does not score"
 
+# Models of another structure stand beside the others.
+: > "$sandbox/calls"
+run --set development --cases 4 --structure fossen
+((status == 0)) || fail "another structure should end in 0, not $status"
+(($(grep -c '^identify .*--structure=fossen ' "$sandbox/calls") == 4)) || fail "models of another structure were not made"
+grep -q '^diagnose .*/model-fossen.json ' "$sandbox/calls" || fail "the other models were not taken"
+[[ -s $set_folder/reports-fossen/004.json ]] || fail "no reports by the other models"
+run --set development --cases 4 --structure cubic
+((status == 2)) || fail "an unknown structure should end in 2, not $status"
+
 # A set simulated once gets its second recordings, but never those of another set.
 run --set development --cases 4 --realised
 ((status == 0)) || fail "simulating again should end in 0, not $status"
