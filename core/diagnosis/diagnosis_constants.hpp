@@ -145,7 +145,7 @@ struct SpectralPeakConstants {
   double smoothing_s = 0.6;          ///< s, half width of the filter of the rows
   std::size_t least_half_width = 2;  ///< rows, of a filter of third degree
   double quantile = 0.4;             ///< 1, of the half minutes' powers, that counts
-  double highest_hz = 1.0;           ///< Hz, of a periodogram, convention
+  double highest_hz = 1.6;           ///< Hz, of a periodogram, above what short waves are met with
   std::size_t first_harmonic = 2;    ///< of a block; below it Hann's taper sees the mean
   double least_power_gain = 2e-3;    ///< 1, of the filter, at a frequency that counts
   std::array<double, 3> log_widths = {0.1, 0.2, 0.3};  ///< 1, sd of the logarithm of frequency

@@ -32,7 +32,7 @@ std::array<Eigen::ArrayXd, 3> QuantileSpectrum(
     const std::vector<std::array<Eigen::ArrayXd, 3>>& half_minutes);
 
 /// Of every whole half minute of each segment of the sharpened recording, at the multiples of its
-/// inverse up to 1 Hz.
+/// inverse up to kDiagnosis.spectral_peak.highest_hz.
 AccelerationSpectra AccelerationSpectraOf(const PreparedDataset& recording,
                                           const AugmentedModel& boat);
 
