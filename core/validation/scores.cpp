@@ -58,7 +58,7 @@ void VelocityErrorSums::Add(const Nu& start, const Nu& truth, const Nu& predicte
   }
 }
 
-std::array<OneStepScore, 3> VelocityErrorSums::OneStepScores() const {
+std::array<OneStepScore, 3> VelocityErrorSums::OfOneStep() const {
   std::array<OneStepScore, 3> scores;
   for (std::size_t j = 0; j < scores.size(); ++j) {
     scores[j] = {of_model_[j].R2(), of_model_[j].Mae(), of_constant_velocity_[j].R2()};
@@ -66,7 +66,7 @@ std::array<OneStepScore, 3> VelocityErrorSums::OneStepScores() const {
   return scores;
 }
 
-std::array<FreeRunScore, 3> VelocityErrorSums::FreeRunScores(const Nu& noise) const {
+std::array<FreeRunScore, 3> VelocityErrorSums::OfFreeRuns(const Nu& noise) const {
   const Velocity noise_floor = ToArray(noise);
   std::array<FreeRunScore, 3> scores;
   for (std::size_t j = 0; j < scores.size(); ++j) {
@@ -88,7 +88,7 @@ FreeRunScores FreeRunSums::Scores(const PreparedDataset& dataset, double horizon
   scores.horizon_s = horizon_s;
   scores.windows = windows_;
   if (windows_ == 0) return scores;
-  scores.velocity = velocities_.FreeRunScores(dataset.nu_noise);
+  scores.velocity = velocities_.OfFreeRuns(dataset.nu_noise);
   scores.position_rmse_m = std::sqrt(squared_distance_m2_ / static_cast<double>(windows_));
   return scores;
 }

@@ -64,9 +64,9 @@ class VelocityErrorSums {
   /// `start`: the velocity from which the prediction was made.
   void Add(const Nu& start, const Nu& truth, const Nu& predicted);
 
-  std::array<OneStepScore, 3> OneStepScores() const;
+  std::array<OneStepScore, 3> OfOneStep() const;
   /// `noise`: PreparedDataset::nu_noise.
-  std::array<FreeRunScore, 3> FreeRunScores(const Nu& noise) const;
+  std::array<FreeRunScore, 3> OfFreeRuns(const Nu& noise) const;
 
  private:
   std::array<ErrorSums, 3> of_model_;

@@ -96,7 +96,7 @@ std::array<OneStepScore, 3> ScoreOneStep(const PreparedDataset& dataset,
   free_runs.RunAll(1, [&](std::size_t first, const auto& predicted) {
     sums.Add(dataset.rows[first].nu, dataset.rows[first + 1].nu, predicted[1].nu);
   });
-  return sums.OneStepScores();
+  return sums.OfOneStep();
 }
 
 template <class FreeRuns>

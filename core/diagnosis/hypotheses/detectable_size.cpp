@@ -30,7 +30,7 @@ class ParameterShift {
         metric_(problem.metric),
         scale_(scale),
         error_model_(ErrorModelOf(problem.runs, problem.nominal.boat)),
-        own_(error_model_({})),
+        own_(problem.recording.errors),
         own_squared_gap_(SquaredGap(own_)),
         is_nominal_(own_squared_gap_ <= squared_limit.value_or(0.0)) {}
 
@@ -69,7 +69,7 @@ class ParameterShift {
   const ResidualMetric& metric_;
   const Eigen::VectorXd& scale_;
   ErrorModel error_model_;
-  Eigen::MatrixXd own_;  ///< errors of the nominal boat on the recording
+  const Eigen::MatrixXd& own_;  ///< errors of the nominal boat on the recording
   double own_squared_gap_ = 0.0;
   bool is_nominal_ = false;  ///< a nominal day may leave as much
 };
